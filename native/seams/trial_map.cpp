@@ -18,6 +18,11 @@ namespace {
 // Bounds for nearly collapsed faces, so that one of them does not outweigh all others.
 constexpr double max_qc = 1000;
 constexpr double max_log2_scale = 16;
+/// Of the grid on which faces are measured: coarse beside the rounding errors of maps, which differ from processor to
+/// processor, so that what is equal by symmetry stays equal.
+constexpr double unit_of_measures = 0x1p-20;
+
+double on_grid(double measure) { return std::round(measure / unit_of_measures) * unit_of_measures; }
 
 /// Sums up the triangles of each face; for a quad, those of one split.
 void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mapped) {
@@ -38,8 +43,8 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
   for (std::size_t face = 0; face < chart.faces.size(); ++face) {
     const double area = mapped.area[face];
     const double scale = area > 0 ? 0.5 * std::log2(std::abs(image[face]) / area) : 0;
-    mapped.log2_scale.push_back(std::clamp(scale, -max_log2_scale, max_log2_scale));
-    mapped.qc[face] = area > 0 ? mapped.qc[face] / area : 1;
+    mapped.log2_scale.push_back(on_grid(std::clamp(scale, -max_log2_scale, max_log2_scale)));
+    mapped.qc[face] = area > 0 ? on_grid(mapped.qc[face] / area) : 1;
   }
 }
 
@@ -106,7 +111,8 @@ double longer_side(const TrialMap& mapped) {
       for (const int v : loop) border.push_back(mapped.z[v]);
     }
     const Rectangle smallest = smallest_rectangles(convex_hull(std::move(border)), 0).front();
-    return std::max(smallest.width, smallest.height);
+    // In single precision, so that rounding does not decide.
+    return static_cast<double>(static_cast<float>(std::max(smallest.width, smallest.height)));
   });
 }
 
