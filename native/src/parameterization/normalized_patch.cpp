@@ -25,6 +25,13 @@ std::vector<T> joined(const std::vector<T>& first, const std::vector<T>& second)
   return result;
 }
 
+/// Whether no triangle is flipped. Usually so, and much faster than to count.
+bool are_all_positive(const NormalizedPatch& patch, const ComplexVector& z) {
+  const auto end = patch.triangles.end() - static_cast<std::ptrdiff_t>(patch.n_virtual);
+  return std::all_of(patch.triangles.begin(), end,
+                     [&](const std::array<int, 3>& t) { return signed_area(z[t[0]], z[t[1]], z[t[2]]) > 0; });
+}
+
 }  // namespace
 
 NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Positions>& positions, bool fill_holes) {
@@ -83,12 +90,14 @@ Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z
 }
 
 int n_flipped(const NormalizedPatch& patch, const ComplexVector& z) {
-  const auto end = patch.triangles.end() - static_cast<std::ptrdiff_t>(patch.n_virtual);
-  // Usually none is, and this test is much faster.
-  const bool are_positive = std::all_of(patch.triangles.begin(), end, [&](const std::array<int, 3>& t) {
-    return signed_area(z[t[0]], z[t[1]], z[t[2]]) > 0;
-  });
-  return are_positive ? 0 : chart_distortion(patch, z).n_flipped();
+  return are_all_positive(patch, z) ? 0 : chart_distortion(patch, z).n_flipped();
+}
+
+int n_flipped_of_triangulation(const NormalizedPatch& patch, const ComplexVector& z) {
+  if (are_all_positive(patch, z)) return 0;
+  const Distortion distortion = chart_distortion(patch, z);
+  return static_cast<int>(std::count_if(distortion.triangulation.begin(), distortion.triangulation.end(),
+                                        [&](int t) { return distortion.flipped[static_cast<std::size_t>(t)]; }));
 }
 
 bool may_cover_itself(const NormalizedPatch& patch, const ComplexVector& z) {

@@ -35,8 +35,10 @@ ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexV
 /// Distortion of a map (chart vertices,) in 3D, without virtual triangles.
 Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z);
 
-/// The number of its flipped triangles.
+/// The number of its flipped triangles, those of both splits of quads.
 int n_flipped(const NormalizedPatch& patch, const ComplexVector& z);
+/// The same, of one split of each quad (Distortion::triangulation): convex in the map or not, it need not be flipped.
+int n_flipped_of_triangulation(const NormalizedPatch& patch, const ComplexVector& z);
 
 /// Whether the border allows a map (chart vertices,) without clockwise triangles to overlap itself (map_degree.h).
 bool may_cover_itself(const NormalizedPatch& patch, const ComplexVector& z);

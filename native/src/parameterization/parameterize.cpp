@@ -140,7 +140,7 @@ void remark_on_folds(const SolveTask& task, PatchMap& map) {
   const auto is_said = [](const Step& step) { return step.kind == StepKind::still_flipped; };
   if (!(is_shaped || task.options.fold_free) || std::any_of(steps.begin(), steps.end(), is_said)) return;
   const StepKind kind = is_shaped ? StepKind::folds : StepKind::still_flipped;
-  Step step = counted(kind, n_flipped(*task.patch.problem.patch, map.result.z));
+  Step step = counted(kind, n_flipped_of_triangulation(*task.patch.problem.patch, map.result.z));
   step.constraint = constraint_of(task.options);
   if (step.constraint == Constraint::none && (is_shaped || task.is_held())) step.constraint = Constraint::pins;
   if (step.count > 0) map.add(step);
