@@ -586,6 +586,13 @@ def test_a_ply_with_lines_of_windows(tmp_path):
     assert content.count(b"\n") == content.count(b"\r\n")
 
 
+def test_a_ply_that_begins_with_capitals(tmp_path):
+    path = save(tmp_path / "m.ply", ply(PLAIN, "ascii").replace(b"ply", b"PLY", 1))
+    content, mesh = with_uv(path)
+    assert np.abs(mesh.corner_uv - UV).max() < 1e-7
+    assert content.startswith(b"PLY\n") and assets.read(path).warnings == []
+
+
 # Memory
 
 

@@ -58,7 +58,7 @@ _NAMES = {
 _ORDERS = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
 _FLOATS = ("f4", "f8")
 # Of header lines.
-_WITHOUT_MEANING = ("ply", "comment", "obj_info", "end_header")
+_WITHOUT_MEANING = ("comment", "obj_info", "end_header")
 _INDICES = ("vertex_indices", "vertex_index")
 # Names of UVs: per corner in MeshLab; per vertex in Blender, MeshLab and others.
 _TEXTURE = "texnumber"
@@ -161,7 +161,7 @@ class PlyAsset(OneMeshAsset):
 
     def _read_header(self) -> None:
         data = self._data
-        if data[:3] != b"ply":
+        if data[:3].lower() != b"ply":
             raise AssetError(f"{self.path}:1: a PLY file begins with 'ply'.")
         end = data.find(b"end_header")
         if end < 0:
@@ -171,7 +171,7 @@ class PlyAsset(OneMeshAsset):
         self._order: str | None = "?"
         self._unknown: list[str] = []
         self._elements: list[Element] = []
-        for number, line in enumerate(self._header):
+        for number, line in enumerate(self._header[1:], 1):
             words = line.decode("ascii", errors="replace").split()
             try:
                 if words[:1] == ["format"]:
