@@ -33,7 +33,7 @@ constexpr std::int64_t tried_vertices = 200000;
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
     : options_(&options), piece_(std::move(seams), options, stage.mesh_area), stage_(stage), changed_(!stage.refined) {}
 
-SeamEdges Cutter::step(double longest, const Progress& progress) {
+SeamEdges Cutter::cut(double longest, const Progress& progress) {
   SeamEdges accepted;
   if (!quality().solved) {
     // Fallbacks are only for charts that cannot be halved: on isosurfaces of 3,000 faces with handles they took half a
@@ -52,13 +52,15 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     accepted = part_defects(longest, progress);
     exhausted_ = exhausted_ && accepted.empty();  // new charts have new cuts
   }
-  if (accepted.empty() && quality().solved) {
-    if (changed_ || options_->shortest) take_back(progress);
-    part_strips(longest, progress);
-  }
   changed_ = changed_ || !accepted.empty();
   finished_ = accepted.empty();
   return accepted;
+}
+
+void Cutter::conclude(double longest, const Progress& progress) {
+  if (!quality().solved) return;
+  if (changed_ || options_->shortest) take_back(progress);
+  part_strips(longest, progress);
 }
 
 void Cutter::settle(const Progress& progress) {

@@ -38,11 +38,12 @@ class Cutter {
 
   /// Solves the piece with its present seams. Throws Cancelled.
   void solve(const Progress& progress) { piece_.solve({}, progress); }
-  /// Adds the next cuts to seams(), together not longer than `longest`, and returns them. If there are none, it takes
-  /// seams back, returns nothing and is finished(). Throws Cancelled.
-  SeamEdges step(double longest, const Progress& progress);
-  /// Instead of step(), for seams found in another way: parts charts with defects, takes seams back, and halves strips.
-  /// Throws Cancelled.
+  /// Adds the next cuts to seams(), together not longer than `longest`, and returns them. If there are none, it returns
+  /// nothing and is finished(). Throws Cancelled.
+  SeamEdges cut(double longest, const Progress& progress);
+  /// After the last cut(): takes seams back, if there are new ones, and halves strips. Throws Cancelled.
+  void conclude(double longest, const Progress& progress);
+  /// For seams found in another way: parts charts with defects, takes seams back, and halves strips. Throws Cancelled.
   void settle(const Progress& progress);
   /// Cuts rings whole that are cut but for a narrow hinge, where that lowers the functional. Throws Cancelled.
   void complete_rings(const Progress& progress);
@@ -62,6 +63,8 @@ class Cutter {
   const MapQuality& quality() const { return piece_.quality(); }
   /// The value of the functional.
   double value() const { return piece_.value(); }
+  /// Its terms for seams and islands.
+  double seams_value() const { return piece_.seams_value(); }
   /// What the search wants least in the end: the value; for the shortest seams, without the distortion within the
   /// limits. Infinite with defects.
   double rating() const;

@@ -54,7 +54,8 @@ class PieceSearch {
   /// Makes the cuts that topology needs, of any length, and solves. Throws Cancelled.
   void begin(const Progress& progress);
   /// Makes the next cuts, of total length `longest` at most, or moves on to the next finer copy. Precondition: begin()
-  /// was called, and the search is not finished(). Throws Cancelled.
+  /// was called, the search is not finished(), and `longest` is finite if, and only if,
+  /// SeamSuggestionOptions::max_length is. Throws Cancelled.
   void step(double longest, const Progress& progress);
   bool finished() const { return !cutter_; }
 
@@ -81,7 +82,12 @@ class PieceSearch {
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled) const;
   std::unique_ptr<Cutter> without_fill(std::unique_ptr<Cutter> found, const Progress& progress) const;
-  void take_unfolded(double longest, const Progress& progress);
+  void drop_fill();
+  void unfold();
+  bool is_beaten(const Cutter& search, double rival) const;
+  bool is_unfolded(const Progress& progress);
+  void take_unfolded(const Progress& progress);
+  double unfolding_bonus() const;
   void take_loops(double longest, const Progress& progress);
   void take_grid(const PieceSeams& uncut, const Progress& progress);
   void take_if_better(std::unique_ptr<Cutter> other, double bonus = 1);
@@ -96,7 +102,9 @@ class PieceSearch {
   std::vector<std::unique_ptr<CoarsePiece>> levels_;  ///< copies still to be searched, each coarser than the one before
   std::optional<FilledPiece> filled_;                 ///< the piece if it has small holes and copies, without those
   std::unique_ptr<Cutter> cutter_;
-  double bonus_ = 1;  ///< of its seams, by which they are rated better
+  std::unique_ptr<Cutter> unfolded_;      ///< with the seams of a rigid unfolding, until they are rated
+  double least_of_unfolding_ = infinity;  ///< the cost of those seams, over the root of the area
+  double bonus_ = 1;                      ///< of its seams, by which they are rated better
   std::vector<Cut> cuts_;
   double length_ = 0;
   LimitStages stages_;

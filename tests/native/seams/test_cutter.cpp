@@ -81,6 +81,13 @@ bool is_sound(const TrialMaps& charts) {
          std::all_of(charts.begin(), charts.end(), [](const auto& mapped) { return defective_faces(*mapped).empty(); });
 }
 
+/// The next cuts; once there are none, what follows them.
+SeamEdges step(Cutter& cutter, double longest) {
+  SeamEdges cut = cutter.cut(longest, {});
+  if (cut.empty()) cutter.conclude(longest, {});
+  return cut;
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("cutter");
@@ -97,7 +104,7 @@ TEST_CASE("where only the mean QC is beyond its limit cuts have to pay for their
     cutter.solve({});
     const double before = cutter.quality().mean_qc;
     const double uncut = cutter.seams().length(cutter.seams().edges());
-    while (!cutter.step(unlimited, {}).empty()) {
+    while (!step(cutter, unlimited).empty()) {
     }
     const double length = cutter.seams().length(cutter.seams().edges()) - uncut;
     return std::array<double, 3>{length, before - cutter.quality().mean_qc, cutter.quality().area};
@@ -120,7 +127,7 @@ TEST_CASE("strips longer than the sheet are halved, in the end") {
     stage.sheet_side = sheet_side;
     Cutter cutter(opened(strip, pieces), options, stage);
     cutter.solve({});
-    while (!cutter.finished()) cutter.step(longest, {});
+    while (!cutter.finished()) step(cutter, longest);
     std::vector<double> result;
     for (const auto& mapped : cutter.charts()) result.push_back(longer_side(*mapped));
     return result;
@@ -153,7 +160,7 @@ TEST_CASE("every step lowers the functional, until the limits are met") {
     int steps = 0;
     double before = cutter.value();
     bool was_sound = cutter.is_sound();
-    while (!cutter.step(unlimited, {}).empty()) {
+    while (!step(cutter, unlimited).empty()) {
       ++steps;
       REQUIRE(steps < 100);
       // Charts that cover themselves are parted at any price.
@@ -179,7 +186,7 @@ TEST_CASE("of a large piece whose copy was cut already, less is solved for, and 
       const SeamSuggestionOptions options;
       Cutter cutter(opened(mesh, pieces), options, {is_large ? 100000 : 5000, true, is_large});
       cutter.solve({});
-      while (!cutter.step(unlimited, {}).empty()) {
+      while (!step(cutter, unlimited).empty()) {
       }
       CHECK(is_sound(maps_of(pieces[0], cutter.seams().changed({}, {}))));
       solved[is_large ? 1 : 0] += cutter.solved_vertices();
@@ -199,7 +206,7 @@ TEST_CASE("a piece is not cut within the limits, though that would lower the fun
     Cutter cutter(opened(mesh, pieces), options, stage);
     cutter.solve({});
     REQUIRE(cutter.is_sound());
-    return !cutter.step(unlimited, {}).empty();
+    return !step(cutter, unlimited).empty();
   };
   constexpr double beyond = 4.3;
   constexpr double within = 40;
@@ -220,10 +227,10 @@ TEST_CASE("many places where a chart covers itself are cut in one step, though e
   cutter.solve({});
   REQUIRE(cutter.quality().solved);
   REQUIRE_FALSE(is_sound(maps_of(pieces[0], cutter.seams().changed({}, {}))));
-  CHECK_FALSE(cutter.step(unlimited, {}).empty());
+  CHECK_FALSE(step(cutter, unlimited).empty());
   CHECK(maps_of(pieces[0], cutter.seams().changed({}, {})).size() == 5);
   int steps = 1;
-  while (!cutter.step(unlimited, {}).empty()) ++steps;
+  while (!step(cutter, unlimited).empty()) ++steps;
   CHECK(steps <= 3);
   CHECK(is_sound(maps_of(pieces[0], cutter.seams().changed({}, {}))));
 }
@@ -234,7 +241,7 @@ TEST_CASE("in the end no chart covers itself or has a flipped face, and no seam 
   const SeamSuggestionOptions options;
   Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
-  while (!cutter.step(unlimited, {}).empty()) {
+  while (!step(cutter, unlimited).empty()) {
   }
   CHECK(is_sound(maps_of(pieces[0], cutter.seams().changed({}, {}))));
   CHECK(cutter.quality().energy <= options.energy_limit);
@@ -256,12 +263,12 @@ TEST_CASE("no step is longer than allowed") {
   Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
   const double before = cutter.quality().distortion();
-  CHECK(cutter.step(0.5, {}).empty());
+  CHECK(step(cutter, 0.5).empty());
   CHECK(cutter.finished());
   CHECK(cutter.quality().distortion() == before);
   Cutter other(opened(mesh, pieces), options, {});
   other.solve({});
-  for (SeamEdges cut = other.step(20, {}); !cut.empty(); cut = other.step(20, {})) {
+  for (SeamEdges cut = step(other, 20); !cut.empty(); cut = step(other, 20)) {
     CHECK(other.seams().length(cut) <= 20);
   }
 }
@@ -272,7 +279,7 @@ TEST_CASE("a good map is left alone") {
   const Mesh mesh = bumpy_grid(6, 6);
   Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
-  CHECK(cutter.step(unlimited, {}).empty());
+  CHECK(step(cutter, unlimited).empty());
 }
 
 TEST_CASE("where the first map fails the surface is cut further") {
@@ -283,7 +290,7 @@ TEST_CASE("where the first map fails the surface is cut further") {
   const SeamSuggestionOptions options;
   Cutter cutter(opened(mesh, pieces), options, {});
   cutter.solve({});
-  while (!cutter.step(unlimited, {}).empty()) {
+  while (!step(cutter, unlimited).empty()) {
   }
   CHECK(cutter.quality().solved);
   CHECK(cutter.quality().within_limit >= 0.95);

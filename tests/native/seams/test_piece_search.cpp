@@ -53,8 +53,9 @@ TEST_CASE("a search ends with cuts along edges of the piece, first what topology
 }
 
 TEST_CASE("no cut is longer than it may be, but for what topology needs") {
-  const Searched searched(spiky_grid(2, 8));
+  Searched searched(spiky_grid(2, 8));
   for (const double longest : {0.0, infinity}) {
+    searched.options.max_length = longest;
     PieceSearch search(searched.view, 0);
     search.begin({});
     while (!search.finished()) search.step(longest, {});
