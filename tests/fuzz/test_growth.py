@@ -15,13 +15,16 @@ LIMIT = 6.0
 # unfolding tests each facet of a fan against others whose boxes all meet at the hub: 8.7, n^2 in the end, for which
 # pieces of more than 8,000 facets are not unfolded. A pipe seen from above lies on itself, and up to a fixed number of
 # pairs of each triangle are tested for overlaps, of which the smaller size has fewer; teeth that fold need more rounds.
-# Of spikes whose feet are anywhere along them, a vertex meets the slabs of more of them where there are more.
+# Of spikes whose feet are anywhere along them, a vertex meets the slabs of more of them where there are more. The boxes
+# of 500 islands fill the first square that is tried; from 1,000 on, shelves are tried, too.
 LIMITS = {
     "border/suggest_seams": 10.0,
     "border/suggest_cuts": 10.0,
     "alternating/suggest_seams": 8.0,
     "alternating/suggest_cuts": 8.0,
     "duplicate_corners/suggest_seams": 8.0,
+    "duplicate_corners/suggest_cuts": 8.0,
+    "islands/pack_boxes": 10.0,
     "valence/pack_boxes": 8.0,
     "valence/suggest_cuts": 9.0,
     "pipe/relax": 8.0,
